@@ -1,0 +1,5 @@
+/* nothing.c - a program that does nothing: what starting a process costs by itself. */
+int main(void)
+{
+    return 0;
+}

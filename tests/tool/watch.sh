@@ -1,0 +1,2 @@
+# pcgc watch, with files that are really saved.
+python3 "$ROOT/tests/tool/watch.py"
